@@ -17,6 +17,7 @@
 
 #include "evaluation/run/tried_effects.h"
 #include "model/column_map.h"
+#include "model/input/cell_text.h"
 #include "model/input_error.h"
 
 namespace halyard {

@@ -32,8 +32,8 @@ foreach(place cable joint motor sensor)
 endforeach()
 
 compile_together(halyard_model model
-  arm_log.cpp arm_model.cpp column_map.cpp homing.cpp input/text_file.cpp log.cpp memory_limit.cpp
-  model_file.cpp
+  arm_log.cpp arm_model.cpp column_map.cpp homing.cpp input/cell_text.cpp input/text_file.cpp log.cpp
+  machine/memory_limit.cpp model_file.cpp
   output/file_lock.cpp output/folder_lock.cpp output/locked_file.cpp output/number_text.cpp output/output_files.cpp
   output/read_files.cpp output/unfinished.cpp output/utf8.cpp
   xml/arm_checks.cpp xml/field_reader.cpp xml/model_writer.cpp)
@@ -47,7 +47,7 @@ compile_together(halyard_plant simulation
 compile_together(halyard_plant own_chain integrators/rosenbrock_integrator.cpp integrators/step_matrix.cpp newton_euler_arm.cpp)
 
 compile_together(halyard_estimators filters
-  built_in.cpp distributions.cpp eigen_modes.cpp estimator.cpp estimator_options.cpp
+  built_in.cpp eigen_modes.cpp estimator.cpp estimator_options.cpp
   filters/arm_filter.cpp filters/camera_filter.cpp filters/disturbance_filter.cpp filters/ekf.cpp
   filters/fixed_lag_smoother.cpp filters/gaussian_filter.cpp filters/kinematics.cpp filters/sr_ukf.cpp
   filters/start_readings.cpp filters/unknown_constant.cpp log_sample.cpp)

@@ -135,8 +135,9 @@ struct Diagnosis {
 const char* verdict_word(Diagnosis::Verdict verdict);
 
 /// Diagnoses a model from training logs. The hold-out can only veto: if the revised model predicts a joint worse there
-/// than the given model, the numbers that move the joints return to their given values; if a joint is still worse, no
-/// effect is named. Without a hold-out, the last third of each training log is held out.
+/// than the given model, numbers return to their given values and the others are fitted again: first those that move
+/// this joint and that the training hardly determines, then all that move joints (holdout/adoption.h). If a joint is
+/// still worse, no effect is named. Without a hold-out, the last third of each training log is held out.
 /// An event at an instant of the training says nothing about another log: the hold-out log is predicted with it, at the
 /// same time of its own clock, or without it, whichever leaves less error.
 /// Outliers of all logs are left out, and told in log_findings.

@@ -12,7 +12,7 @@
 
 namespace halyard {
 
-/// The most numbers that are measured at a time: the encoders of motors and joints.
+/// The largest number of values that are measured at a time: the encoders of motors and joints.
 inline constexpr int kMaxReadings = 2 * kMaxJoints;
 /// They have their memory in themselves, so that an update takes none from the heap. Their layout does not depend on
 /// the compiler's flags.

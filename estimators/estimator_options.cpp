@@ -4,17 +4,16 @@
 #include <cmath>
 #include <sstream>
 
-#include "model/column_map.h"
+#include "model/input/cell_text.h"
 #include "model/input_error.h"
+#include "model/output/number_text.h"
 
 namespace halyard {
 namespace {
 
 std::string range_text(double lower, double upper) {
-  std::ostringstream text;
-  if (std::isinf(upper)) text << "of at least " << lower;
-  else text << "from " << lower << " to " << upper;
-  return text.str();
+  if (std::isinf(upper)) return "of at least " + with_digits(lower, 6);
+  return "from " + with_digits(lower, 6) + " to " + with_digits(upper, 6);
 }
 
 }  // namespace

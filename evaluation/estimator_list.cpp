@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/column_map.h"
+#include "model/input/cell_text.h"
 #include "model/input_error.h"
 
 namespace halyard {

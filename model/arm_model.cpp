@@ -145,4 +145,8 @@ ArmNumber named_number(ArmParameters<double>& arm, std::size_t index) {
   return found.value();
 }
 
+double named_value(const ArmParameters<double>& arm, std::size_t index) {
+  return named_number(const_cast<ArmParameters<double>&>(arm), index).get();  // which only reads
+}
+
 }  // namespace halyard

@@ -13,7 +13,8 @@
 
 namespace halyard {
 
-/// PD control of one motor at the motor shaft: τ = kp (q_m,d - q_m) + kd (q_m,d' - q_m'), |τ| <= limit.
+/// PD control of one motor at the motor shaft: τ = kp e + kd ė, |τ| <= limit, with e = q_m,d - q_m and the backward
+/// difference ė of plant/controller.h.
 struct ControllerParameters {
   double kp = 0;            ///< N m/rad
   double kd = 0;            ///< N m s/rad
@@ -99,5 +100,7 @@ std::vector<ParameterInfo> named_parameters(ArmParameters<double>& arm);
 /// named_parameters(arm)[index].number, without the names of all others. Throws std::bad_optional_access if there is
 /// none.
 ArmNumber named_number(ArmParameters<double>& arm, std::size_t index);
+/// Its value.
+double named_value(const ArmParameters<double>& arm, std::size_t index);
 
 }  // namespace halyard

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "model/input/cell_text.h"
 #include "model/input/text_file.h"
 #include "model/input_error.h"
 #include "model/name_list.h"
@@ -290,7 +291,7 @@ std::string log_csv(const Log& log, const std::string& comment) {
 
   std::string previous;
   for (std::size_t i = 0; i < log.size(); ++i) {
-    std::string time = time_text(log.time[i]);
+    std::string time = time_text(log.clock_start + log.time[i]);
     if (!std::isfinite(log.time[i]) || (i > 0 && (log.time[i] <= log.time[i - 1] || time == previous))) {
       throw std::invalid_argument("write_log: time " + time + " s after " + previous + " s does not increase");
     }

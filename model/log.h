@@ -95,8 +95,9 @@ std::vector<std::string> column_names(const std::filesystem::path& path);
 /// The line of the file log.source that holds a sample, as an editor counts; 0 if it cannot be told.
 std::size_t line_of_sample(const Log& log, std::size_t sample);
 
-/// The text of a log's file: the columns that the log has, in the order of the table above, time with up to 6 decimals,
-/// other values with 9 significant digits. Each line of `comment` becomes a comment line at the top.
+/// The text of a log's file: the columns that the log has, in the order of the table above, time on the clock of the
+/// log's file (clock_start) with up to 6 decimals, other values with 9 significant digits. Each line of `comment`
+/// becomes a comment line at the top.
 ///
 /// Throws std::invalid_argument for a column whose length differs from that of time, for an infinite value, or for
 /// times that do not increase after rounding to 6 decimals.

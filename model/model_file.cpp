@@ -1,6 +1,7 @@
 #include "model/model_file.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -55,6 +56,14 @@ void read_dh(const XmlElement& dh, Joint& joint) {
   set_frame(joint, R, Rx * Eigen::Vector3d(dh.number("a", "m"), 0, dh.number("d", "m")));
 }
 
+/// In the sense of least squares (orthogonal Procrustes problem). One that is as exact as its digits stays as it is.
+Matrix3 nearest_rotation(const Matrix3& R) {
+  constexpr double kExact = 1e-14;
+  if ((R * R.transpose()).isApprox(Matrix3::Identity(), kExact)) return R;
+  const Eigen::JacobiSVD<Matrix3> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
 void read_frame(const XmlElement& frame, Joint& joint) {
   frame.only({"xyz", "rpy", "matrix"});
   if (frame.has("rpy") == frame.has("matrix")) frame.fail("expected one of rpy and matrix; give one rotation");
@@ -67,6 +76,7 @@ void read_frame(const XmlElement& frame, Joint& joint) {
     if (!(R * R.transpose()).isApprox(Matrix3::Identity(), 1e-5) || R.determinant() < 0) {
       frame.fail("matrix", "expected a rotation matrix, row by row; its rows are not orthonormal and right-handed");
     }
+    R = nearest_rotation(R);
   } else {
     const std::vector<double> rpy = frame.numbers("rpy", "rad", 3);
     for (const double angle : rpy) check_angle(frame, "rpy", angle);
@@ -130,19 +140,12 @@ void read_range(const XmlElement& range, const char* unit, JointDescription& des
 }
 
 Tolerances read_tolerances(const XmlElement& element, Tolerances tolerances) {
-  element.only({"length", "mass", "com", "inertia", "stiffness", "friction", "smoothing", "coupling", "torque_scale"});
-  const auto read = [&](const char* name, double& value, const char* unit = "") {
-    value = element.number_or(name, value, unit, Sign::non_negative);
-  };
-  read("length", tolerances.length);
-  read("mass", tolerances.mass);
-  read("com", tolerances.com);
-  read("inertia", tolerances.inertia);
-  read("stiffness", tolerances.stiffness);
-  read("friction", tolerances.friction);
-  read("smoothing", tolerances.smoothing);
-  read("coupling", tolerances.coupling);
-  read("torque_scale", tolerances.torque_scale);
+  XmlNames names;
+  for_each_tolerance([&](const char* name, double Tolerances::*) { names.push_back(name); });
+  element.only(names);
+  for_each_tolerance([&](const char* name, double Tolerances::*member) {
+    tolerances.*member = element.number_or(name, tolerances.*member, "", Sign::non_negative);
+  });
   return tolerances;
 }
 

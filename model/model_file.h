@@ -18,7 +18,7 @@ ArmModel read_model(const std::filesystem::path& path);
 ArmModel parse_model(const std::string& xml, const std::string& source);
 
 /// Reads an <effects> element of a model file or of another file that places effects on an arm, after those that the
-/// model has. Throws InputError, also if they change the arm to one that cannot be, such as one with negative friction.
+/// model has. Throws InputError, also if they change the arm to an impossible one, such as one with negative friction.
 std::vector<PlacedEffect> read_effects(const XmlElement& effects, const ArmModel& model);
 
 /// The model as XML, from which read_model restores every number to the last bit.

@@ -3,8 +3,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 #include "plant/rigid_arm.h"
+#include "transmission/body_inertia.h"
 
 namespace halyard {
 namespace {
@@ -14,15 +16,26 @@ void check_finite(const double* x, int size) {
     throw std::runtime_error("a rate of the arm's state is not finite");
 }
 
+void check_inertias(const ArmParameters<double>& arm) {
+  for (int k = 0; k < arm.n; ++k)
+    if (find_inertia_fault(principal_moments(arm.joint[k])) != InertiaFault::none)
+      throw std::invalid_argument("link " + std::to_string(k + 1) +
+                                  ": no body has this inertia: each principal moment must be at least 0, and at most "
+                                  "the sum of the others");
+}
+
+std::unique_ptr<RigidArm> make_chain(const DriveTrain& drive, Engine engine) {
+  check_inertias(drive.arm());
+  return engine == Engine::simbody ? make_simbody_arm(drive) : make_newton_euler_arm(drive);
+}
+
 /// Whether the terms contain q' = v of joint k.
 bool moves(DriveTerms terms, int k) { return terms != DriveTerms::first_cable || k == 0; }
 
 }  // namespace
 
 ArmPlant::ArmPlant(const ArmParameters<double>& nominal, const std::vector<PlacedEffect>& effects, Engine engine)
-    : drive_(nominal, effects),
-      engine_(engine),
-      chain_(engine == Engine::simbody ? make_simbody_arm(drive_) : make_newton_euler_arm(drive_)) {}
+    : drive_(nominal, effects), engine_(engine), chain_(make_chain(drive_, engine)) {}
 
 ArmPlant::~ArmPlant() = default;
 

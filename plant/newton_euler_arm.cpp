@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 #include "model/rigid_chain.h"
 #include "plant/lanes/plant_kernels.h"
@@ -9,24 +7,9 @@
 namespace halyard {
 namespace {
 
-/// As Simbody does.
-void check_inertias(const ArmParameters<double>& arm) {
-  for (int k = 0; k < arm.n; ++k) {
-    const double* I = arm.joint[k].inertia;
-    const double rounding = 1e-9 * (I[0] + I[1] + I[2]);
-    for (int i = 0; i < 3; ++i)
-      if (!(I[i] >= 0 && I[i] <= I[(i + 1) % 3] + I[(i + 2) % 3] + rounding))
-        throw std::invalid_argument("link " + std::to_string(k + 1) +
-                                    ": no body has this inertia: each of xx, yy, zz must be at most the sum of the "
-                                    "others");
-  }
-}
-
 class NewtonEulerArm : public RigidArm {
  public:
-  explicit NewtonEulerArm(const DriveTrain& drive) : drive_(drive), kernels_(plant_kernels().front()) {
-    check_inertias(drive.arm());
-  }
+  explicit NewtonEulerArm(const DriveTrain& drive) : drive_(drive), kernels_(plant_kernels().front()) {}
 
   void derivative(double time_s, const double* y, double* y_dot) override {
     const int n = arm().n;

@@ -27,6 +27,11 @@ enum class IntegratorKind {
   simbody_cpodes,  ///< Simbody's CPodes
 };
 
+/// True for Simbody's own integrators. They need Engine::simbody, and have no absolute tolerance.
+inline bool is_of_simbody(IntegratorKind kind) {
+  return kind == IntegratorKind::simbody_rkm || kind == IntegratorKind::simbody_cpodes;
+}
+
 struct IntegratorOptions {
   IntegratorKind kind = IntegratorKind::automatic;
   double relative_tolerance = 1e-6;
@@ -104,8 +109,9 @@ void check_scenario(const Scenario& scenario);
 Scenario read_scenario(const std::filesystem::path& path, const std::filesystem::path& robot = {});
 
 /// The text of a scenario file for the folder `folder`, which read_scenario() reads as this scenario again. The robot
-/// must be that of the model file `model`: neither changes of its numbers nor effects are written. Throws
-/// std::invalid_argument for samples that were not read from a file.
+/// must be that of the model file `model`, and the controller must assume the same: neither changes of its numbers nor
+/// effects are written. Throws std::invalid_argument for what no file can say: samples that were not read from one, and
+/// noise of the joints' forces.
 std::string scenario_xml(const Scenario& scenario, const std::filesystem::path& model,
                          const std::filesystem::path& folder);
 

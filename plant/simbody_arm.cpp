@@ -68,13 +68,12 @@ SimTK::MassProperties mass_properties(const JointParameters<double>& j, int k) {
   try {
     const SimTK::Inertia central(I[0], I[1], I[2], I[3], I[4], I[5]);
     return SimTK::MassProperties(j.mass, com, central.shiftFromMassCenter(com, j.mass));
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
     if (j.mass == 0)
       throw std::invalid_argument("link " + std::to_string(k + 1) +
                                   ": has inertia and no mass, which Simbody cannot compute; give it a mass, or take "
                                   "engine=\"halyard\"");
-    throw std::invalid_argument("link " + std::to_string(k + 1) +
-                                ": no body has this inertia: each of xx, yy, zz must be at most the sum of the others");
+    throw std::invalid_argument("link " + std::to_string(k + 1) + ": Simbody refuses its inertia: " + error.what());
   }
 }
 

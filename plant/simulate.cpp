@@ -9,7 +9,7 @@
 
 #include "model/homing.h"
 #include "model/input_error.h"
-#include "model/memory_limit.h"
+#include "model/machine/memory_limit.h"
 #include "model/output/number_text.h"
 #include "model/xml/arm_checks.h"
 #include "plant/controller.h"
@@ -82,22 +82,6 @@ ArmParameters<double> homed_arm(const Scenario& scenario) {
 }
 
 Engine engine_of(const Scenario& scenario) { return scenario.engine.value_or(Engine::simbody); }
-
-bool needs_simbody(IntegratorKind kind) {
-  return kind == IntegratorKind::simbody_rkm || kind == IntegratorKind::simbody_cpodes;
-}
-
-/// An effect at the command stage may look back at past commands, whose slope has corners. The error estimate of
-/// rosenbrock misses corners: with a delay it is off by 7e-6 rad, dirk by 1e-7 (RAVEN-II, sines).
-bool may_look_back(const PlacedEffect& e) { return e.effect->stages() & static_cast<unsigned>(EffectStage::command); }
-
-IntegratorOptions integrator_of(const Scenario& scenario) {
-  IntegratorOptions options = scenario.integrator;
-  if (options.kind != IntegratorKind::automatic) return options;
-  options.kind =
-      std::ranges::any_of(scenario.robot.effects, may_look_back) ? IntegratorKind::dirk : IntegratorKind::rosenbrock;
-  return options;
-}
 
 std::unique_ptr<ArmPlant> make_plant(const Scenario& scenario) {
   try {
@@ -247,7 +231,7 @@ void check_integrator(const Scenario& scenario) {
     throw InputError(place(scenario) + "the integrator's relative tolerance must be from 1e-14 to below 1");
   if (!(options.absolute_tolerance >= kLeastAbsolute) || !std::isfinite(options.absolute_tolerance))
     throw InputError(place(scenario) + "the integrator's absolute tolerance must be at least 1e-15");
-  if (needs_simbody(options.kind) && engine_of(scenario) != Engine::simbody)
+  if (is_of_simbody(options.kind) && engine_of(scenario) != Engine::simbody)
     throw InputError(place(scenario) + "an integrator of Simbody's needs engine=\"simbody\" of the scenario");
 }
 
@@ -285,7 +269,7 @@ void check_changed_inertia(const Scenario& scenario) {
 }  // namespace
 
 Scenario faster(Scenario scenario) {
-  if (!scenario.engine && !needs_simbody(scenario.integrator.kind)) scenario.engine = Engine::halyard;
+  if (!scenario.engine && !is_of_simbody(scenario.integrator.kind)) scenario.engine = Engine::halyard;
   return scenario;
 }
 
@@ -349,7 +333,7 @@ SimulationResult simulate(const Scenario& scenario, const std::function<void(dou
   const std::unique_ptr<ArmPlant> plant = make_plant(scenario);
   const Eigen::VectorXd start = starting_state(scenario, *plant);
   const std::unique_ptr<Integrator> integrator =
-      with_place(scenario, [&] { return make_integrator(*plant, integrator_of(scenario), 0, start); });
+      with_place(scenario, [&] { return make_integrator(*plant, scenario.integrator, 0, start); });
   ControlLoop loop(scenario);
   SimulationResult result{.measured = empty_log(scenario, ticks + 1, /*with_velocity=*/false),
                           .truth = empty_log(scenario, ticks + 1, /*with_velocity=*/true),

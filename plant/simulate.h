@@ -10,8 +10,8 @@ namespace halyard {
 /// Energy of a run since its start, J: input = dissipated + stored.
 struct EnergyBalance {
   double input = 0;       ///< work of motor torques and external loads
-  double dissipated = 0;  ///< by friction and cable damping
-  double stored = 0;      ///< change of kinetic, gravity and elastic energy
+  double dissipated = 0;  ///< by friction, cable damping and effects; with what effects store, less what they give
+  double stored = 0;      ///< change of kinetic, gravity and elastic energy of the arm itself
 };
 
 struct SimulationResult {
@@ -28,7 +28,8 @@ void check_memory_of_run(const Scenario& scenario);
 /// Throws InputError if the scenario cannot be run, std::runtime_error if the integration fails (time in the message).
 SimulationResult simulate(const Scenario& scenario, const std::function<void(double)>& progress = {});
 
-/// The same as a lab logs it that knows the arm by this model: encoders whose zero the model does not know are homed.
+/// simulate(), and then the zeros of the encoders which `model` does not know are found by homing, as a lab does that
+/// knows the arm by this model.
 SimulationResult simulate_homed(const Scenario& scenario, const ArmModel& model,
                                 const std::function<void(double)>& progress = {});
 

@@ -88,7 +88,8 @@ struct ArmParameters {
   int n = 0;                                  ///< joints, 1..kMaxJoints
   T gravity[3] = {T(-9.81), T(0.0), T(0.0)};  ///< in the base frame, m/s²
   double payload_point[3] = {0, 0, 0};        ///< in the last link's frame, m
-  /// The base axis along which the gravity of the model is strongest, which a tilt of the base keeps; -1: not tilted.
+  /// The base axis that is most nearly parallel to the model's gravity. gravity_tilt sets it, so that a second tilt is
+  /// about the same axes; -1: not set.
   int vertical_axis = -1;
   JointParameters<T> joint[kMaxJoints];
 };

@@ -79,7 +79,7 @@ struct JointSignals {
   T joint_force = 0.0;           ///< Γ + friction + external, N m | N
   T motor_error = 0.0;           ///< motor encoder's reading minus truth, rad
   T joint_error = 0.0;           ///< joint encoder's reading minus truth, rad | m
-  T joint_acceleration = 0.0;    ///< q'' for the sensors' errors; 0 where nobody tells it, rad/s² | m/s²
+  T joint_acceleration = 0.0;    ///< q'' for the sensors' errors; 0 where it is unknown, rad/s² | m/s²
   T motor_friction_drift = 0.0;  ///< relative change of the motor's friction in time, which friction_drift adds
   T joint_friction_drift = 0.0;  ///< of the joint's
 };
@@ -123,7 +123,7 @@ class Effect {
   /// False if the joint cannot have the effect (no cable, no inboard joint, ...).
   virtual bool applies(const ArmParameters<double>&, int /*joint*/) const { return true; }
   virtual std::vector<EffectParameter> parameters(const ArmParameters<double>&, EffectPlace joint) const = 0;
-  /// Why these parameters, each within its bounds, are none together, and the remedy; empty: nothing.
+  /// Why these parameters, each within its bounds, cannot be combined, and the remedy; empty: they can.
   virtual std::string fault_of(const double* /*p*/) const { return ""; }
   virtual int n_states() const { return 0; }
   /// Typical size of each internal state.

@@ -14,7 +14,7 @@
 
 namespace halyard {
 
-/// Most entries of x and y: they are on the stack, because memory from the heap costs as much as a small f.
+/// Largest size of x and y. They are on the stack, because memory from the heap costs as much as a small f.
 inline constexpr int kMaxJacobian = 128;
 
 /// Fills y and J, which must have the size of the result. f(const Dual* x, Dual* y) writes all of y and is called once

@@ -1,16 +1,16 @@
 #include "app/tour/tour.h"
 
 #include <fmt/core.h>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <mutex>
 
 #include "app/pages/diagnosis/diagnosis_output.h"
-#include "evaluation/first_failure.h"
 #include "model/arm_log.h"
+#include "model/machine/first_failure.h"
 #include "model/model_file.h"
 #include "plant/scenario.h"
 
@@ -54,11 +54,11 @@ class PartsProgress {
 void compute_all(const std::vector<Part>& parts, const StageCallback& tell) {
   PartsProgress progress(parts, tell);
   FirstFailure failure;
-  const oneapi::tbb::blocked_range<std::size_t> each(0, parts.size(), 1);
-  const auto compute = [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
+  const tbb::blocked_range<std::size_t> each(0, parts.size(), 1);
+  const auto compute = [&](const tbb::blocked_range<std::size_t>& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       // A thread that waits within a part helps that part: starting another meanwhile would hold both up.
-      oneapi::tbb::this_task_arena::isolate([&] {
+      tbb::this_task_arena::isolate([&] {
         failure.keep(i, [&] {
           parts[i].compute([&](const std::string& stage, double fraction) { progress.set(i, stage, fraction); });
         });
@@ -66,7 +66,7 @@ void compute_all(const std::vector<Part>& parts, const StageCallback& tell) {
       progress.set_done(i);
     }
   };
-  oneapi::tbb::parallel_for(each, compute, oneapi::tbb::simple_partitioner());
+  tbb::parallel_for(each, compute, tbb::simple_partitioner());
   failure.rethrow();
 }
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "estimators/distributions.h"
+#include "model/statistics/distributions.h"
 #include "model/statistics/quantile.h"
 
 namespace halyard {

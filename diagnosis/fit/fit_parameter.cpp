@@ -79,8 +79,7 @@ double spacing_around(const std::vector<double>& starts, double value) {
 double parameter_value(const Hypothesis& h, const FitParameter& p) {
   if (p.is_past) return h.past_state(*p.effect, p.index);
   if (p.effect) return h.effects[*p.effect].p[p.index];
-  ArmParameters<double> arm = h.nominal;
-  return named_number(arm, p.index).get();
+  return named_value(h.nominal, p.index);
 }
 
 void set_parameter(Hypothesis& h, const FitParameter& p, double value) {

@@ -10,7 +10,7 @@
 #include "diagnosis/fit/ordered_instants.h"
 #include "diagnosis/judgement/decision_rule.h"
 #include "diagnosis/prediction/motion_key.h"
-#include "estimators/distributions.h"
+#include "model/statistics/distributions.h"
 
 namespace halyard {
 namespace {

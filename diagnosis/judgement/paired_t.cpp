@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "estimators/distributions.h"
+#include "model/statistics/distributions.h"
 
 namespace halyard {
 

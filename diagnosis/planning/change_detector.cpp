@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "diagnosis/judgement/judge.h"
-#include "estimators/distributions.h"
 #include "model/input_error.h"
+#include "model/statistics/distributions.h"
 
 namespace halyard {
 

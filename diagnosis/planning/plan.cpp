@@ -1,7 +1,5 @@
 #include "diagnosis/plan.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "diagnosis/explanation/signature.h"
 #include "diagnosis/planning/planner.h"
+#include "model/machine/first_failure.h"
 
 namespace halyard {
 namespace {
@@ -17,7 +16,7 @@ using Shown = Planner::Shown;
 
 std::vector<Shown> show_all(const Planner& planner, const std::function<void()>& one_is_done) {
   std::vector<Shown> shown(planner.candidates().size());
-  tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
+  for_each_in_parallel(shown.size(), [&](std::size_t i) {
     shown[i] = planner.show(planner.candidates()[i]);
     one_is_done();
   });
@@ -60,7 +59,7 @@ std::vector<DetectionLimit> detection_limits(const ArmModel& model, const std::v
   done = 0;
   const bool can_name = !names_nothing(model, logs);
   std::vector<DetectionLimit> limits(shown.size());
-  tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
+  for_each_in_parallel(shown.size(), [&](std::size_t i) {
     limits[i] = among_others(planner, shown[i], shown, can_name);
     say("effects that look alike");
   });

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <limits>
 #include <map>
@@ -18,6 +19,7 @@
 #include "diagnosis/prediction/start/driven_start.h"
 #include "diagnosis/prediction/start/let_down.h"
 #include "diagnosis/record/common_clock.h"
+#include "model/machine/first_failure.h"
 
 namespace halyard {
 namespace {
@@ -137,8 +139,10 @@ class Prediction {
                       [&](std::size_t i) { jobs_[i].motion = motion_key(*jobs_[i].hypothesis, record_); });
     std::map<std::pair<std::size_t, std::vector<double>>, std::size_t> known;
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
-      const auto entry = known.try_emplace({jobs_[i].request, std::move(jobs_[i].motion)}, i).first;
-      jobs_[i].mover = entry->second;
+      jobs_[i].mover = i;
+      if (std::ranges::any_of(jobs_[i].motion, [](double x) { return std::isnan(x); }))
+        continue;  // no key has an order
+      jobs_[i].mover = known.try_emplace({jobs_[i].request, std::move(jobs_[i].motion)}, i).first->second;
     }
   }
 
@@ -323,7 +327,7 @@ std::vector<std::vector<Residuals>> predict_at_once(const std::vector<Prediction
     }
     of_record->add(*hypotheses, residuals[r]);
   }
-  tbb::parallel_for(std::size_t{0}, predictions.size(), [&](std::size_t p) { predictions[p].run(); });
+  for_each_in_parallel(predictions.size(), [&](std::size_t p) { predictions[p].run(); });
   return residuals;
 }
 

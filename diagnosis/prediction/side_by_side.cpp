@@ -46,10 +46,10 @@ void SideBySide::serve_if_all_wait() {
 
 /// In the order of the jobs, so that the lanes are filled alike in every run.
 void SideBySide::serve() {
-  std::ranges::sort(waiting_, {}, &Waiting::job);
-  std::vector<PredictionRequest> all;
-  for (const Waiting* w : waiting_) all.insert(all.end(), w->requests->begin(), w->requests->end());
   try {
+    std::ranges::sort(waiting_, {}, &Waiting::job);
+    std::vector<PredictionRequest> all;
+    for (const Waiting* w : waiting_) all.insert(all.end(), w->requests->begin(), w->requests->end());
     auto residuals = predict_at_once(all);
     auto next = std::make_move_iterator(residuals.begin());
     for (Waiting* w : waiting_) {

@@ -23,11 +23,11 @@ Hypothesis with_own_numbers(Hypothesis h, const Basis& basis) {
 ArmModel with_tolerances_times(double factor, ArmModel model) {
   constexpr double kNearlyUnknown = 0.99;  // a scale of tolerance 1 is unknown
   for (JointDescription& joint : model.joints) {
-    Tolerances& t = joint.tolerances;
-    for (double* const each :
-         {&t.length, &t.mass, &t.com, &t.inertia, &t.stiffness, &t.friction, &t.smoothing, &t.coupling})
-      *each *= factor;
-    if (t.torque_scale < 1) t.torque_scale = std::min(factor * t.torque_scale, kNearlyUnknown);
+    for_each_tolerance([&](const char*, double Tolerances::*member) {
+      double& t = joint.tolerances.*member;
+      if (member != &Tolerances::torque_scale) t *= factor;
+      else if (t < 1) t = std::min(factor * t, kNearlyUnknown);
+    });
   }
   return model;
 }

@@ -5,9 +5,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "estimators/distributions.h"
 #include "estimators/process/arm_models.h"
 #include "estimators/process/static_equilibrium.h"
+#include "model/output/number_text.h"
+#include "model/statistics/distributions.h"
 #include "transmission/coupling.h"
 
 namespace halyard {
@@ -252,7 +253,7 @@ Innovation ArmFilter::correct(const Sample& sample) {
 
 Innovation ArmFilter::update(const Sample& sample) {
   if (!(sample.time_s > track_.time_s))
-    throw std::invalid_argument("filter: time does not increase at " + std::to_string(sample.time_s) + " s");
+    throw std::invalid_argument("filter: time does not increase at " + with_digits(sample.time_s, 12) + " s");
   const bool loses_track = sample.time_s - track_.time_s > options_.restart_gap || is_locked_out(sample);
   if (loses_track) lose_track();
   Innovation innovation;

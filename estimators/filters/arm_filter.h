@@ -9,11 +9,12 @@
 ///              where the exponential step's guard refuses it
 ///   restart    after a gap longer than `restart_gap`, or if the gate has rejected all readings for that long, not
 ///              counting samples without readings: when every motor has been read since then. Until then the joints
-///              rest where they were, uncertain by their ranges. Speed: by two readings of each motor, those of the
-///              start and the next ones; within `max_step` a reading waits until all motors have one. A speed is
-///              uncertain by the joint's range per second until then, and after that if the two readings are farther
-///              apart than `max_step`. A reading that is older than the start is uncertain by this speed, too. The
-///              speed of a joint without a motor stays as uncertain; such a joint starts again where it was
+///              rest where they were, uncertain by their ranges. Speed: from two readings of each motor, those of the
+///              start and the next ones; within `max_step` a reading waits until all motors have one. The standard
+///              deviation of a speed is the joint's range per second until the second reading, and stays so if the two
+///              readings are farther apart than `max_step`. A reading that is older than the start is uncertain by this
+///              speed, too. The speed of a joint without a motor stays as uncertain; such a joint starts again where it
+///              was
 ///   NaN        torque: the last one is held, as it is in a gap, and becomes uncertain (held_torques.h); position of a
 ///              motor: no correction from it
 ///   gate       an innovation that is less probable than 1 - `gate` is not accepted; 1 accepts all

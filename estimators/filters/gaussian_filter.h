@@ -27,8 +27,8 @@ class DiscreteProcess {
   virtual void advance(Eigen::MatrixXd& X) const = 0;
   /// F [n x n] becomes ∂f/∂x at the old x; then x becomes f(x).
   virtual void advance_with_jacobian(Eigen::VectorXd& x, Eigen::MatrixXd& F) const = 0;
-  /// x becomes f(x), and the first n columns of FS [n x any] ∂f/∂x S with the root S of the belief. False: the process
-  /// has no special way to do so, and x has not changed.
+  /// x becomes f(x), and the first n columns of FS [n x any] ∂f/∂x S, where S is the root of the belief with which the
+  /// step began. False: the process has no special way to do so, and x has not changed.
   virtual bool advance_root(Eigen::VectorXd& /*x*/, LaneMatrix& /*FS*/) const { return false; }
   /// The same, and `shift` becomes the mean of f(x ± gamma S_i) - f(x), for a gamma so small that f is quadratic there.
   virtual bool advance_pairs(Eigen::VectorXd& /*x*/, const LaneMatrix& /*S*/, double /*gamma*/, LaneMatrix& /*FS*/,

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "model/output/number_text.h"
+
 namespace halyard {
 
 KinematicsEstimator::KinematicsEstimator(const ArmModel& model)
@@ -27,7 +29,7 @@ void KinematicsEstimator::reset(const Sample& first) {
 Innovation KinematicsEstimator::update(const Sample& sample) {
   const double dt = sample.time_s - time_;
   if (!(dt > 0))
-    throw std::invalid_argument("kinematics: time does not increase at " + std::to_string(sample.time_s) + " s");
+    throw std::invalid_argument("kinematics: time does not increase at " + with_digits(sample.time_s, 12) + " s");
   read(sample);
   estimate_.joint_velocity = (position_ - estimate_.joint_position) / dt;
   estimate_.joint_position = position_;

@@ -3,9 +3,9 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
+#include "model/output/number_text.h"
 #include "transmission/coupling.h"
 
 namespace halyard {
@@ -61,9 +61,7 @@ class ArmOfBelief final : public DiscreteProcess {
     throw std::logic_error("dual UKF: its filters take no Jacobian");
   }
   std::string name_of(int state) const override {
-    std::ostringstream text;
-    text << structure_.state_name(state) << " at " << step_.time_s + step_.dt_s << " s";
-    return text.str();
+    return structure_.state_name(state) + " at " + with_digits(step_.time_s + step_.dt_s, 12) + " s";
   }
 
  private:
@@ -305,7 +303,7 @@ DualStep DualUkf::correct(const EncoderSample& sample, const Eigen::MatrixXd& X,
 DualStep DualUkf::update(const EncoderSample& sample) {
   if (!time_known_) forget_past();
   else if (!(sample.time_s > time_))
-    throw std::invalid_argument("filter: time does not increase at " + std::to_string(sample.time_s) + " s");
+    throw std::invalid_argument("filter: time does not increase at " + with_digits(sample.time_s, 12) + " s");
   if (sample.time_s - time_ > options_.restart_gap) {
     started_ = false;
     latest_.setConstant(std::numeric_limits<double>::quiet_NaN());

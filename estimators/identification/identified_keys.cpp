@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/column_map.h"
 #include "model/drive_ratio.h"
+#include "model/input/cell_text.h"
 #include "model/input_error.h"
 
 namespace halyard {

@@ -7,10 +7,10 @@
 #include <limits>
 #include <utility>
 
-#include "estimators/distributions.h"
 #include "estimators/identification/batch_estimate.h"
 #include "estimators/identification/filter_run.h"
 #include "model/input_error.h"
+#include "model/statistics/distributions.h"
 
 namespace halyard {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
-/// What a curvature m that acts within a step makes of the mean of narrow sigma points x ± d_i:
+/// The shift of the mean of narrow sigma points x ± d_i by a curvature m that acts within a step:
 ///
 ///   ∫ exp(A (h - s)) m(s) ds   from 0 to h
 ///
-/// m is half the second derivative times the variance of what is curved. At rest it falls within
-/// the step, as the square of the stiffest deviations, to what the slow ones leave: a straight line from m(0) to m(h)
-/// overstates its part in the mean 17 times for h λ = 4.4. The integral takes
+/// m is half the second derivative times the variance of what is curved. At rest m falls within the step, because the
+/// stiff components of d decay: a straight line from m(0) to m(h) would overstate the integral, 17 times for h λ = 4.4.
+/// The integral takes
 ///
 ///   m_i(s) = m_i(h) + (m_i(0) - m_i(h)) (V_i(s) - V_i(h)) / (V_i(0) - V_i(h)),   V_i(s) = Σ (exp(A s) d)_i²
 ///

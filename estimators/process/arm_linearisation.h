@@ -9,9 +9,8 @@
 /// M and the slopes may be those of a state shortly before, M_0 and its a_0. Then a = a_0 + M_0⁻¹ (F - (M a_0 + h)),
 /// whose error is the change of M since then times that of a.
 ///
-/// Dual numbers differentiate the transmission in all directions of the state, if it is not plain. Slopes differentiate
-/// the inverse dynamics in the directions of q and q'. Neither passes through the mass matrix, its factors or its
-/// columns.
+/// Dual numbers differentiate the transmission in all directions of the state, if it is not plain. Slopes (slopes.h)
+/// differentiates the inverse dynamics in the directions of q and q'. The mass matrix is not differentiated.
 
 #include "estimators/process/plain/plain_transmission.h"
 #include "estimators/process/slopes.h"

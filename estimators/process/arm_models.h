@@ -1,13 +1,13 @@
 #pragma once
 /// Adapts an arm's process model to the interfaces of gaussian_filter.h: one step, and the motors' readings.
 
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "estimators/filters/gaussian_filter.h"
 #include "estimators/process/exponential_step.h"
 #include "estimators/process/process_model.h"
+#include "model/output/number_text.h"
 
 namespace halyard {
 
@@ -35,9 +35,7 @@ class ArmProcess : public DiscreteProcess {
     model_.advance_with_jacobian(step_, x.data(), F.view());
   }
   std::string name_of(int state) const override {
-    std::ostringstream text;
-    text << model_.state_name(state) << " at " << step_.time_s + step_.dt_s << " s";
-    return text.str();
+    return model_.state_name(state) + " at " + with_digits(step_.time_s + step_.dt_s, 12) + " s";
   }
 
  protected:

@@ -27,22 +27,21 @@
 /// differences are those of the linear F. There, A_2 and f(t + h, x_2 + Γ_0) take the chain as linear
 /// (arm_second_stage.h), so that neither needs a Jacobian at x_2. An effect of a cable may have a kink, such as the
 /// edge of a backlash: a step is smooth if none lies between x and x_2 or within four standard deviations beside them.
-/// In other steps, and with other effects and slack cables, there may be a kink between the points of a pair: the
-/// transmission is evaluated at both (arm_changes.h), and
+/// In other steps, and with other effects and slack cables, there may be a kink between the points of a pair. Then the
+/// transmission is evaluated at both (arm_changes.h), and this F S takes the place of that with the Jacobian:
 ///
 ///   F S   = (d_2 + h φ_2 (N°(t + h, x_2, d_2) - N°(t, x, d))) / γ,   d_2 = E d + h φ_1 N°(t, x, d),   d = γ S
 ///
-/// with the odd part N° of N takes the place of the Jacobian's. N Nᵀ is left out of the covariance: it is of fourth
-/// order.
+/// N° is the odd part of N. N Nᵀ is left out of the covariance: it is of fourth order.
 ///
 /// m is half the mean second derivative of f over the sigma points. At rest it falls within the step; mean_shift.h has
 /// the integral.
 ///
 /// The rigid chain changes slowly: within a step it is taken as linear. Beside the slopes of cables and friction its
 /// own are small, as is its curvature: a step takes both, and the masses, from an earlier one of the last 10 ms, if it
-/// can. It also keeps A and the φ functions, if it is as long as theirs or a half, quarter, ... of it, and the slopes
-/// have not changed much: A_0 = ∂f/∂x at x may be off by 1e-2 / h. f(t, x) is new in every step, and D and N are what f
-/// is more than this A makes of it. With an A of an earlier step the mean is of second order, not of third.
+/// can. It also keeps A and the φ functions of an earlier step if its length is that step's divided by a power of two,
+/// and if A_0 = ∂f/∂x at x differs from A by less than 1e-2 / h. f(t, x) is always new, and D and N are the parts of f
+/// that are not linear in this A. With an A of an earlier step the mean is of second order, not of third.
 ///
 /// How far A_0 is off, the rates of friction and cables say if the process is plain (excess rate, arm_second_stage.h),
 /// else the matrix (distance(), phi_functions.h). Beyond 1e-3 / h the step follows B = A_0 - A: the part h B (x_2 - x)

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "estimators/eigen_modes.h"
 #include "estimators/process/standstill.h"
 #include "model/input_error.h"
+#include "model/output/number_text.h"
 #include "transmission/jacobian.h"
 
 namespace halyard {
@@ -113,18 +113,16 @@ int ProcessModel::substeps(double dt_s) const {
   const double needed = substeps_needed(dt_s);
   const double allowed = std::floor(kMaxSubsteps * std::max(1.0, dt_s / kLongStep));
   if (needed <= allowed) return static_cast<int>(needed);
-  std::ostringstream text;
-  text << "process model: a step of " << dt_s << " s would need " << needed << " sub-steps (at most " << allowed
-       << ") for " << stiffest_state() << ", which settles at " << stiffest_rate_
-       << " 1/s at standstill; take shorter steps, a larger smoothing speed of its friction, or less damping";
-  throw std::runtime_error(text.str());
+  throw std::runtime_error("process model: a step of " + with_digits(dt_s, 6) + " s would need " +
+                           with_digits(needed, 6) + " sub-steps (at most " + with_digits(allowed, 6) + ") for " +
+                           stiffest_state() + ", which settles at " + with_digits(stiffest_rate_, 6) +
+                           " 1/s at standstill; take shorter steps, a larger smoothing speed of its friction, or less "
+                           "damping");
 }
 
 void ProcessModel::throw_not_finite(double time_s, int state) const {
-  std::ostringstream text;
-  text << "process model: " << state_names_[state] << " is not finite at " << time_s
-       << " s; check the model's parameters and the log's torques there";
-  throw std::runtime_error(text.str());
+  throw std::runtime_error("process model: " + state_names_[state] + " is not finite at " + with_digits(time_s, 12) +
+                           " s; check the model's parameters and the log's torques there");
 }
 
 void ProcessModel::advance(const Step& step, double* x) const {

@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
+#include "model/output/number_text.h"
 #include "transmission/coupling.h"
 #include "transmission/jacobian.h"
 
@@ -111,11 +111,10 @@ Eigen::VectorXd static_equilibrium(const ProcessModel& process, double time_s, c
   }
   int k = 0;
   (F + held).cwiseAbs().maxCoeff(&k);
-  std::ostringstream text;
-  text << "static equilibrium: none found for the motor angles at " << time_s << " s: joint " << k + 1
-       << " is left with a force of " << F(k) + held(k)
-       << "; check its cable's stiffness and the motor encoder's offset";
-  throw std::runtime_error(text.str());
+  throw std::runtime_error("static equilibrium: none found for the motor angles at " + with_digits(time_s, 12) +
+                           " s: joint " + std::to_string(k + 1) + " is left with a force of " +
+                           with_digits(F(k) + held(k), 6) +
+                           "; check its cable's stiffness and the motor encoder's offset");
 }
 
 }  // namespace halyard

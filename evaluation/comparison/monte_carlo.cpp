@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "evaluation/comparison/compare.h"
-#include "evaluation/first_failure.h"
 #include "model/input_error.h"
+#include "model/machine/first_failure.h"
 #include "model/statistics/quantile.h"
 #include "plant/simulate.h"
 

@@ -6,8 +6,8 @@
 #include <atomic>
 
 #include "estimators/identification/identify.h"
-#include "evaluation/first_failure.h"
 #include "model/input_error.h"
+#include "model/machine/first_failure.h"
 #include "model/model_file.h"
 #include "plant/simulate.h"
 #include "plant/trajectory.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "estimators/distributions.h"
+#include "model/statistics/distributions.h"
 
 namespace halyard {
 namespace {

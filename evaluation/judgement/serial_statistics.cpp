@@ -7,7 +7,7 @@
 #include <limits>
 #include <unsupported/Eigen/FFT>
 
-#include "estimators/distributions.h"
+#include "model/statistics/distributions.h"
 
 namespace halyard {
 namespace {

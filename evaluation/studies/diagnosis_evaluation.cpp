@@ -14,8 +14,8 @@
 #include "diagnosis/diagnosis_details.h"
 #include "diagnosis/explanation/view_sentence.h"
 #include "diagnosis/log_check/own_readings.h"
-#include "evaluation/first_failure.h"
 #include "evaluation/studies/diagnosis_evidence.h"
+#include "model/machine/first_failure.h"
 
 namespace halyard {
 namespace {

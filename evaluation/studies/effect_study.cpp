@@ -5,9 +5,9 @@
 #include <span>
 #include <stdexcept>
 
-#include "evaluation/first_failure.h"
 #include "evaluation/judgement/error_statistics.h"
 #include "evaluation/run/contained_run.h"
+#include "model/machine/first_failure.h"
 #include "plant/simulate.h"
 
 namespace halyard {

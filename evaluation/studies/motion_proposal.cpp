@@ -1,7 +1,6 @@
 #include "evaluation/studies/motion_proposal.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -11,7 +10,9 @@
 #include <numbers>
 #include <random>
 #include <stdexcept>
+#include <system_error>
 
+#include "model/machine/first_failure.h"
 #include "model/output/number_text.h"
 #include "plant/simulate.h"
 #include "plant/trajectory.h"
@@ -122,14 +123,17 @@ SeparatingMotion separating_motion(const Scenario& given, const Log& given_log, 
   };
   std::vector<Tried> tried(kMotions);
   std::atomic<int> done{0};
-  tbb::parallel_for(0, kMotions, [&](int i) {
+  for_each_in_parallel(kMotions, [&](std::size_t motion) {
+    const int i = static_cast<int>(motion);
     try {
       tried[i].log = planned_log(random_motion(given, i + 1), joint_sensor);
       tried[i].separation = separation(given.robot, {tried[i].log}, first, second);
+    } catch (const std::system_error&) {
+      throw;
     } catch (const std::runtime_error&) {
       tried[i].separation.cosine = 1;  // a motion that the arm cannot follow, or that shows nothing, is none
     }
-    progress("motions that separate", static_cast<double>(++done) / kMotions);
+    if (progress) progress("motions that separate", static_cast<double>(++done) / kMotions);
   });
   double least = best.given.cosine;
   for (int i = 0; i < kMotions; ++i) {

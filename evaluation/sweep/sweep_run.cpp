@@ -1,9 +1,9 @@
 #include "evaluation/sweep/sweep_run.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for_each.h>
-#include <oneapi/tbb/task_arena.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for_each.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -13,12 +13,12 @@
 #include <string_view>
 
 #include "evaluation/comparison/compare.h"
-#include "evaluation/first_failure.h"
 #include "evaluation/run/contained_run.h"
 #include "evaluation/sweep/measures/sweep_limits.h"
 #include "evaluation/sweep/parameters/estimator_option.h"
 #include "evaluation/sweep/sweep_store.h"
 #include "model/input_error.h"
+#include "model/machine/first_failure.h"
 #include "model/name_list.h"
 #include "plant/simulate.h"
 
@@ -212,7 +212,6 @@ void run_sweep(const Sweep& sweep, const fs::path& folder, const SweepRunOptions
   const std::vector<std::size_t> todo = points_to_do(sweep.grid, folder, options);
 
   CellJournal journal(folder, sweep.grid, options.shard);
-  namespace tbb = oneapi::tbb;
   const int jobs = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
   std::atomic<std::size_t> done = 0;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "estimators/distributions.h"
+#include "model/statistics/distributions.h"
 
 namespace halyard {
 namespace {

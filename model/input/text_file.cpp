@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "model/input_error.h"
-#include "model/memory_limit.h"
+#include "model/machine/memory_limit.h"
 #include "model/output/read_files.h"
 
 namespace halyard {

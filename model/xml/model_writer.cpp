@@ -104,16 +104,10 @@ void write_joint(Writer& xml, const Joint& j, int k, const JointDescription& des
   write_fields(xml, "friction", j);
   write_fields(xml, "encoders", j);
   xml.element("range", {{"lower", description.lower}, {"upper", description.upper}, {"home", description.home}});
-  const Tolerances& t = description.tolerances;
-  xml.element("tolerances", {{"length", t.length},
-                             {"mass", t.mass},
-                             {"com", t.com},
-                             {"inertia", t.inertia},
-                             {"stiffness", t.stiffness},
-                             {"friction", t.friction},
-                             {"smoothing", t.smoothing},
-                             {"coupling", t.coupling},
-                             {"torque_scale", t.torque_scale}});
+  xml.open("tolerances");
+  for_each_tolerance(
+      [&](const char* name, double Tolerances::*member) { xml.attribute(name, description.tolerances.*member); });
+  xml.close();
   xml.close();
 }
 

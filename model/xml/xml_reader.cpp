@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/column_map.h"
+#include "model/input/cell_text.h"
 #include "model/input/text_file.h"
 #include "model/input_error.h"
 #include "model/name_list.h"
@@ -29,13 +29,6 @@ std::string one_of(const char* what, const XmlNames& names) {
 
 bool contains(const XmlNames& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\n";
-  const auto first = text.find_first_not_of(kBlank);
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) + 1 - first);
-}
-
 struct Suffix {
   std::string_view unit, name;
   double si;
@@ -45,9 +38,9 @@ constexpr std::array kSuffixes = {Suffix{"rad", "deg", std::numbers::pi / 180}, 
 /// Numbers between blanks, with an optional suffix as the last word; nothing if the text is anything else.
 std::optional<std::vector<double>> parse_numbers(std::string_view text, std::string_view unit) {
   std::vector<std::string_view> words;
-  for (std::string_view rest = trimmed(text); !rest.empty();) {
+  for (std::string_view rest = trim(text); !rest.empty();) {
     words.push_back(rest.substr(0, rest.find_first_of(" \t\r\n")));
-    rest = trimmed(rest.substr(words.back().size()));
+    rest = trim(rest.substr(words.back().size()));
   }
   double si = 1;
   for (const Suffix& suffix : kSuffixes) {
@@ -97,11 +90,11 @@ std::string reason(const tinyxml2::XMLDocument& xml) {
 }  // namespace
 
 XmlElement XmlElement::root_of(const std::string& xml, const std::string& source) {
-  if (trimmed(xml).empty()) throw InputError(source + ": is empty; give an XML file in UTF-8");
+  if (trim(xml).empty()) throw InputError(source + ": is empty; give an XML file in UTF-8");
   if (xml.find('\0') != xml.npos) throw InputError(source + ": is not text; give an XML file in UTF-8");
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  std::string_view start = trimmed(xml);
-  if (start.starts_with(kByteOrderMark)) start = trimmed(start.substr(kByteOrderMark.size()));
+  std::string_view start = trim(xml);
+  if (start.starts_with(kByteOrderMark)) start = trim(start.substr(kByteOrderMark.size()));
   if (!start.starts_with('<'))
     throw InputError(source + ":1: is no XML: it does not begin with '<'; give the path of an XML file");
   auto document = std::make_shared<Document>();
@@ -176,8 +169,8 @@ void XmlElement::only_children(const XmlNames& children) const {
   for (const tinyxml2::XMLNode* node = element_->FirstChild(); node; node = node->NextSibling()) {
     if (const tinyxml2::XMLElement* element = node->ToElement()) {
       if (!contains(children, element->Name())) fail_child(element, children);
-    } else if (node->ToText() && !trimmed(node->Value()).empty()) {
-      fail("text " + in_quotes(trimmed(node->Value())) + ": expected none here; values are attributes, name=\"value\"");
+    } else if (node->ToText() && !trim(node->Value()).empty()) {
+      fail("text " + in_quotes(trim(node->Value())) + ": expected none here; values are attributes, name=\"value\"");
     }
   }
 }
@@ -197,7 +190,7 @@ std::vector<std::pair<std::string, std::string>> XmlElement::attributes() const 
 std::string XmlElement::text(std::string_view attribute) const {
   const char* found = element_->Attribute(std::string(attribute).c_str());
   if (!found) fail_missing(attribute, "a text");
-  if (trimmed(found).empty()) fail(attribute, "expected a text that is not blank");
+  if (trim(found).empty()) fail(attribute, "expected a text that is not blank");
   const auto is_control = [](unsigned char c) {
     return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
   };
@@ -255,7 +248,7 @@ std::vector<double> XmlElement::text_numbers(std::string_view unit, std::size_t 
   if (const auto* attribute = element_->FirstAttribute()) fail(attribute->Name(), one_of("attribute", {}));
   auto values = parse_numbers(text, unit);
   if (!values || values->empty() || (count != 0 && values->size() != count)) {
-    fail("text " + in_quotes(trimmed(text)) + ": expected " + expected_numbers(unit, count));
+    fail("text " + in_quotes(trim(text)) + ": expected " + expected_numbers(unit, count));
   }
   return *std::move(values);
 }
@@ -264,7 +257,7 @@ std::int64_t XmlElement::integer(std::string_view attribute, std::int64_t lower,
   const std::string expected = "a whole number from " + std::to_string(lower) + " to " + std::to_string(upper);
   const char* found = element_->Attribute(std::string(attribute).c_str());
   if (!found) fail_missing(attribute, expected);
-  const std::string_view text = trimmed(found);
+  const std::string_view text = trim(found);
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || value < lower || value > upper) {
@@ -285,7 +278,7 @@ bool XmlElement::flag_or(std::string_view attribute, bool fallback) const {
 std::size_t XmlElement::index_of(std::string_view attribute, const XmlNames& names) const {
   const char* found = element_->Attribute(std::string(attribute).c_str());
   if (!found) fail_missing(attribute, "one of " + listed(names));
-  const auto name = std::ranges::find(names, std::string(trimmed(found)));
+  const auto name = std::ranges::find(names, std::string(trim(found)));
   if (name == names.end()) fail(attribute, "expected one of " + listed(names));
   return name - names.begin();
 }

@@ -35,10 +35,10 @@ std::unique_ptr<Integrator> make_simbody_integrator(ArmPlant& plant, const Integ
 std::unique_ptr<Integrator> make_sundials_integrator(ArmPlant& plant, const IntegratorOptions& options, double time_s,
                                                      const Eigen::VectorXd& y);
 
-/// From here on a tolerance is none.
+/// A state with a tolerance of this size or more is not controlled.
 inline constexpr double kUncontrolled = 1e30;
-/// The absolute tolerance of each state, [size], for that of positions, which a motor has behind its gear: at its shaft
-/// it is gear_ratio times as large. kUncontrolled for the energy meters.
+/// The absolute tolerance of each state, [size], from that of joint positions: motor angles get it times gear_ratio,
+/// rates 1000 times as much as their positions, and the energy meters kUncontrolled.
 Eigen::VectorXd absolute_tolerances(const DriveTrain& drive, double tolerance);
 
 /// Throws the std::runtime_error of an integration that failed, one line.

@@ -1,6 +1,6 @@
 #pragma once
-/// Encoders: reading = truth + sensor error (Transmission::sensor_errors()), rounded to the resolution. Who wants their
-/// noise adds it to the sensor errors before, as simulate() does.
+/// Encoders: reading = truth + sensor error (Transmission::sensor_errors()), rounded to the resolution. Noise is
+/// not added here: the caller adds it to the sensor errors before, as simulate() does.
 
 #include <Eigen/Core>
 

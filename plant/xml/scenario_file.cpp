@@ -119,9 +119,7 @@ ArmModel read_robot(const std::filesystem::path& path, const ArmParameters<doubl
 void read_integrator(const XmlElement& element, IntegratorOptions& options) {
   element.only({"treatment", "relative_tolerance", "absolute_tolerance"});
   options.kind = element.choice_or("treatment", options.kind, words_of(options.kind));
-  const bool is_simbodys =
-      options.kind == IntegratorKind::simbody_rkm || options.kind == IntegratorKind::simbody_cpodes;
-  if (is_simbodys && element.has("absolute_tolerance"))
+  if (is_of_simbody(options.kind) && element.has("absolute_tolerance"))
     element.fail("absolute_tolerance", "an integrator of Simbody's has only a relative tolerance; remove it");
   options.relative_tolerance = element.number_or("relative_tolerance", options.relative_tolerance, "", Sign::positive);
   options.absolute_tolerance = element.number_or("absolute_tolerance", options.absolute_tolerance, "", Sign::positive);

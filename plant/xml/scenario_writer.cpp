@@ -15,6 +15,8 @@ class ScenarioWriter {
   explicit ScenarioWriter(const fs::path& folder) : folder_(fs::absolute(folder)) {}
 
   std::string written(const Scenario& scenario, const fs::path& model) {
+    if (!scenario.noise.joint_force.empty())
+      throw std::invalid_argument("scenario_xml: noise of joint forces cannot be written");
     xml_.PushHeader(false, true);
     xml_.OpenElement("scenario");
     text("name", scenario.name);
@@ -81,8 +83,7 @@ class ScenarioWriter {
     xml_.OpenElement("integrator");
     if (options.kind != IntegratorKind::automatic) text("treatment", word_for(options.kind));
     number("relative_tolerance", options.relative_tolerance);
-    if (options.kind != IntegratorKind::simbody_rkm && options.kind != IntegratorKind::simbody_cpodes)
-      number("absolute_tolerance", options.absolute_tolerance);
+    if (!is_of_simbody(options.kind)) number("absolute_tolerance", options.absolute_tolerance);
     xml_.CloseElement();
   }
 

@@ -9,6 +9,7 @@
 
 #include "estimators/process/noise.h"
 #include "model/input_error.h"
+#include "model/output/number_text.h"
 #include "model/rigid_chain.h"
 #include "plugins/host/loader.h"
 #include "transmission/coupling.h"
@@ -303,10 +304,10 @@ std::vector<std::string> kalman_faults(const std::string& name_or_path) {
     const double std_deviation = std::sqrt(P(position, position));
     if (!(std::abs(e.joint_position(0) - x(position)) <= 1e-9))
       return {"Kalman: the position at sample " + std::to_string(i) + " is off by " +
-              std::to_string(1e9 * (e.joint_position(0) - x(position))) + " nm"};
+              with_digits(1e9 * (e.joint_position(0) - x(position)), 6) + " nm"};
     if (!(std::abs(e.joint_position_std(0) / std_deviation - 1) <= 1e-6))
       return {"Kalman: the deviation at sample " + std::to_string(i) + " is " +
-              std::to_string(e.joint_position_std(0) / std_deviation) + " times the right one"};
+              with_digits(e.joint_position_std(0) / std_deviation, 6) + " times the right one"};
   }
   return {};
 }

@@ -2,7 +2,7 @@
 
 #include "bench/diagnosis/summary/acceptance.h"
 #include "bench/diagnosis/summary/calibration.h"
-#include "estimators/distributions.h"
+#include "model/statistics/distributions.h"
 #include "tests/bench/trials.h"
 
 namespace halyard::blind {

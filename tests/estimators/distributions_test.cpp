@@ -1,4 +1,4 @@
-#include "estimators/distributions.h"
+#include "model/statistics/distributions.h"
 
 #include <gtest/gtest.h>
 

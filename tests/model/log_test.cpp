@@ -120,6 +120,11 @@ TEST(ReadLog, ClockThatBeganLongBeforeCountsFromTheFirstSample) {
   EXPECT_EQ(read_text(kHeader + "12.5,1,2\n").time[0], 12.5);
 }
 
+TEST(WriteLog, KeepsTheClockThatTheLogWasReadWith) {
+  const Log log = read_text(kHeader + "1763700000.25,1,2\n1763700000.5,1,2\n");
+  EXPECT_TRUE(log_csv(log).ends_with("\n1763700000.25,1,2\n1763700000.5,1,2\n")) << log_csv(log);
+}
+
 TEST(ReadLog, SaysWhatIsWrongWithTheFile) {
   const auto path = temporary_path();
   std::filesystem::remove(path);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -49,11 +50,15 @@ TEST(ModelFields, EachIsWrittenAndReadBack) {
       const double by = field.part == "link" && field.name == "inertia" ? 0 : 1e-7;  // a body has not any inertia
       const auto change = [&](auto& entry) {
         using Entry = std::remove_reference_t<decltype(entry)>;
-        if constexpr (std::is_same_v<Entry, double>) entry = entry * (1 + 1e-6) + by;  // a rotation stays one
+        if constexpr (std::is_same_v<Entry, double>) entry = entry * (1 + 1e-6) + by;
         else if constexpr (std::is_same_v<Entry, CableLaw>) entry = CableLaw::linear;
         else if constexpr (std::is_same_v<Entry, TorqueSource>) entry = TorqueSource::measured;
       };
       for_each_entry(change, value);
+      if (field.name == "matrix") {  // only a rotation is read back as it is
+        double* const R = &model.nominal.joint[k].frame_R[0][0];
+        std::ranges::copy(std::array{0, 0, 1, 1, 0, 0, 0, 1, 0}, R);
+      }
       const std::string name = std::to_string(k + 1).append(".").append(field.part).append(".").append(field.name);
       const ArmModel again = parse_model(model_to_xml(model), "again.xml");
       const auto expected = fields_of(model.nominal);

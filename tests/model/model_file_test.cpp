@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -123,6 +124,16 @@ TEST(ModelFile, RollPitchYawTurnAboutFixedAxes) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) EXPECT_NEAR(joint.frame_R[i][j], R[i][j], 3e-16);
   }
+}
+
+TEST(ModelFile, AMatrixTypedWithFewDigitsBecomesTheNearestRotation) {
+  const std::string typed = "0.866025 -0.5 0 0.5 0.866025 0 0 0 1";  // a turn of 30 degrees
+  const ArmModel model = parse_model(replaced("rpy=\"10 20 30 deg\"", "matrix=\"" + typed + "\""), "arm.xml");
+  const double c = std::cos(std::numbers::pi / 6), s = std::sin(M_PI / 6), R[3][3] = {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) EXPECT_NEAR(model.nominal.joint[1].frame_R[i][j], R[i][j], 3e-7);
+  Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> found(&model.nominal.joint[1].frame_R[0][0]);
+  EXPECT_LT((found * found.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-15);
 }
 
 /// All numbers of a joint; padding does not count.

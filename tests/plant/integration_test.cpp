@@ -58,10 +58,27 @@ TEST(Integration, OfARigidDriveCarriesTheRotorThroughTheSquareOfTheRatio) {
   integrator->advance(t);
   const double inertia = 0.5 * 0.3 * 0.3 + 1e-12 + 2e-5 * ratio * ratio;
   const Eigen::VectorXd& y = integrator->state();
-  // A parabola: a third-order method is exact up to rounding and the Newton tolerance.
+  // A parabola: methods of the third and fourth order are exact up to rounding and the Newton tolerance.
   EXPECT_NEAR(y(0), 0.5 * ratio * torque / inertia * t * t, 1e-6);
   EXPECT_NEAR(y(2 + plant.layout().input_energy), torque * ratio * y(0), 1e-6);
   EXPECT_NEAR(plant.stored_energy(t, y.data()), torque * ratio * y(0), 1e-6);
+}
+
+/// Where the arm of the pendulum is after 0.1 s, with these effects.
+Eigen::VectorXd after_a_while(IntegratorKind kind, const std::vector<PlacedEffect>& effects) {
+  ArmPlant plant(pendulum(0.5, 0.3), effects);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(plant.layout().size());
+  y(0) = 1;
+  const auto integrator = make_integrator(plant, {.kind = kind}, 0, y);
+  integrator->advance(0.1);
+  return integrator->state();
+}
+
+TEST(Integration, OfTheAutomaticKindIsDirkIfAnEffectMayLookBackAndRosenbrockIfNot) {
+  const PlacedEffect delay = place_effect(*find_effect("delay"), pendulum(0.5, 0.3), kWholeArm);
+  EXPECT_EQ(after_a_while(IntegratorKind::automatic, {}), after_a_while(IntegratorKind::rosenbrock, {}));
+  EXPECT_EQ(after_a_while(IntegratorKind::automatic, {delay}), after_a_while(IntegratorKind::dirk, {delay}));
+  EXPECT_NE(after_a_while(IntegratorKind::dirk, {}), after_a_while(IntegratorKind::rosenbrock, {}));
 }
 
 Scenario sines(double duration) {

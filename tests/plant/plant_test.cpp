@@ -214,7 +214,8 @@ TEST(ArmPlant, RefusesAnInertiaThatNoBodyHas) {
     FAIL() << "took it";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "link 3: no body has this inertia: each of xx, yy, zz must be at most the sum of the others");
+                 "link 3: no body has this inertia: each principal moment must be at least 0, and at most the sum of "
+                 "the others");
   }
 }
 

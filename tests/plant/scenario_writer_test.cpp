@@ -107,6 +107,12 @@ TEST(ScenarioWriter, WritesHowThePlantIsComputed) {
   EXPECT_EQ(chosen.integrator.kind, IntegratorKind::simbody_rkm);
 }
 
+TEST(ScenarioWriter, RefusesNoiseOfTheJointsForces) {
+  Scenario s = raven_scenario();
+  s.noise.joint_force = {0.1, 0.1, 0.1};
+  EXPECT_THROW(scenario_xml(s, kRaven, "."), std::invalid_argument);
+}
+
 TEST(ScenarioWriter, RefusesSamplesThatAreInNoFile) {
   Scenario s = raven_scenario();
   s.trajectory[0] = {.kind = JointTrajectory::Kind::samples, .sample_time = {0, 1}, .sample_position = {0, 0}};

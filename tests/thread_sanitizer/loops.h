@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-namespace oneapi::tbb {
+namespace tbb {
 
 namespace loops {
 
@@ -133,6 +133,4 @@ namespace info {
 inline int default_concurrency() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 }  // namespace info
 
-}  // namespace oneapi::tbb
-
-namespace tbb = oneapi::tbb;
+}  // namespace tbb

@@ -15,8 +15,8 @@ enum class Signal { motor_angle, motor_rate, joint_position, joint_rate };
 ///   stretch       it replaces s.stretch by a function b(x) of itself, and s.stretch_rate by the rate of b
 ///   cable force   it adds to both cable forces alike a function of s.stretch
 ///
-/// It may act at several of these places. Each function may change in time. As friction is, those at motor and joint
-/// are smooth beyond the smoothing speeds of the joint; b may have kinks.
+/// It may act at several of these places. Each function may change in time. Those at motor and joint are
+/// smooth, as friction is: near speed zero they change over the smoothing speeds of the joint. b may have kinks.
 class OneSignalEffect {
  public:
   virtual ~OneSignalEffect() = default;

@@ -28,7 +28,7 @@ inline double typical_stretch(const JointParameters<double>& j) {
   return std::max(std::max(j.tension, friction) / j.stiffness, 1e-9);
 }
 
-/// m. A gap of a cable is some hundredths of its capstan. A gear's, with a radius of 1, is about what its teeth yield.
+/// m: 3 % of the capstan's radius, at most ten typical stretches. The latter is for gears, whose radius is 1.
 inline double typical_half_gap(const JointParameters<double>& j) {
   return std::min(0.03 * j.capstan_radius, 10 * typical_stretch(j));
 }

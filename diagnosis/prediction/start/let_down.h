@@ -2,9 +2,9 @@
 /// How an arm comes to the start of a record. What happened before is not known. From what the motors do at the first
 /// sample the most plausible past follows:
 ///
-///   let down   from unstretched cables onto them, with the motors held. The arm stops again and again, the later the
-///              longer after the last stop, so that it comes to rest without a swing. What the cables remember of
-///              loading (hysteresis, slack, a dead zone) is then as after a start without haste
+///   let down   the arm is integrated from unstretched cables with the motors held (dynamic relaxation with kinetic
+///              damping): its speed is set to zero at intervals that grow, so that it comes to rest without a swing.
+///              What the cables remember of loading (hysteresis, slack, a dead zone) is then as after a slow start
 ///   run in     of a record that starts in motion (start_of_motion.h), as after a hole of a log: for kRunIn with the
 ///              accelerations that the motors have at the first sample, the joints as fast as they. Stretches,
 ///              frictions and loops are then those of this motion

@@ -1,7 +1,7 @@
 #include "evaluation/sweep/measures/sweep_limits.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/task_arena.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "diagnosis/plan.h"
 #include "evaluation/studies/motion_proposal.h"
-#include "model/column_map.h"
+#include "model/input/cell_text.h"
 #include "model/input_error.h"
 #include "transmission/effect.h"
 
@@ -67,7 +67,7 @@ std::vector<std::vector<std::vector<double>>> limits_of(const std::vector<SweepE
   const Log log = planned_log(planned_scenario(scenario, model), true);
   // A thread that waits for a part of this point must not begin another one, which would need its own memory.
   const std::vector<DetectionLimit> found =
-      oneapi::tbb::this_task_arena::isolate([&] { return detection_limits(model, {log}); });
+      tbb::this_task_arena::isolate([&] { return detection_limits(model, {log}); });
   std::vector<std::vector<std::vector<double>>> limits;
   for (const SweepEffect& effect : effects) {
     auto& joints = limits.emplace_back(std::size_t(model.n()), std::vector<double>{kNoLimit, kNoLimit});

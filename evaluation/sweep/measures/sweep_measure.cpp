@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "evaluation/comparison/compare.h"
-#include "model/column_map.h"
+#include "model/input/cell_text.h"
 #include "model/input_error.h"
 
 namespace halyard {

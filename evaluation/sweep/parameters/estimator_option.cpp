@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "model/column_map.h"
+#include "model/input/cell_text.h"
 #include "model/input_error.h"
 #include "model/xml/xml_reader.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-#include "estimators/distributions.h"
+#include "model/statistics/distributions.h"
 #include "tests/support/small_evidence.h"
 
 namespace halyard {

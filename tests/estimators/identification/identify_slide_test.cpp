@@ -6,10 +6,10 @@
 #include <limits>
 #include <set>
 
-#include "estimators/distributions.h"
 #include "estimators/identification/batch_estimate.h"
 #include "estimators/identification/filter_run.h"
 #include "estimators/identification/identify.h"
+#include "model/statistics/distributions.h"
 #include "tests/estimators/identification/linear_slide.h"
 #include "tests/support/message_of.h"
 

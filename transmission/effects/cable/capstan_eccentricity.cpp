@@ -3,7 +3,7 @@
 
 /// A ratio that varies with the capstan's angle θ = q_m / N, as with a capstan whose axis is off its centre:
 ///
-///   x' = x + r_m (e_c sin θ + e_s (1 - cos θ)),   motor's lever r_m (1 + e_c cos θ + e_s sin θ) = r_m + ∂x'/∂θ
+///   x' = x + r_m (e_c sin θ + e_s (1 - cos θ)),   motor's lever ∂x'/∂θ = r_m (1 + e_c cos θ + e_s sin θ)
 ///
 ///   e_c, e_s   `cosine` and `sine` of the variation, relative to the radius      -
 ///

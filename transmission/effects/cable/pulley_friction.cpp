@@ -4,13 +4,14 @@
 
 /// Friction of the cable on its pulleys. It grows with tension and load, but not with speed:
 ///
-///   F = μ (2 T_0 + |g|) sign(s')
-///   g_motor = g + σ F(motor's cable speed),   g_joint = g - (1 - σ) F(joint's cable speed)
+///   F(v, v_s) = μ (2 T_0 + |g|) tanh(v / v_s)
+///   g_motor = g + σ F(q_m', v_m),   g_joint = g - (1 - σ) F(q_c', v_l)
 ///
 ///   μ      friction coefficient, wrap angle included       -
 ///   σ      share of the friction on the motor's side        -
 ///   g      force difference of the two runs                 N
-///   s'     speed of the cable on that side                   m/s
+///   q_m'   rate of the motor, v_m its smoothing speed       rad/s
+///   q_c'   rate of the joint's path, coupling included, v_l the joint's smoothing speed       rad/s | m/s
 ///
 /// Source: Miyasaka et al., "Measurement of the cable-pulley Coulomb and viscous friction for a
 /// cable-driven surgical robotic system", IROS 2015.

@@ -3,8 +3,8 @@
 #include "transmission/friction.h"
 
 /// Friction that changes in time, as in a drive that warms up. The Coulomb level and viscous coefficient of the motor
-/// are multiplied by 1 + g, those of the joint by 1 + σ g. The part that is elastic before it slides (presliding.h)
-/// follows:
+/// are multiplied by 1 + g, those of the joint by 1 + σ g; so is friction that is elastic before it slides
+/// (presliding.h). The drift is
 ///
 ///   g = max(-1, α + ρ (1 - exp(-λ t)) / λ),   t >= 0
 ///

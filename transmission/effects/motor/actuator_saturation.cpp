@@ -36,9 +36,9 @@ class ActuatorSaturation : public EffectOf<ActuatorSaturation> {
   template <class T>
   void on_command(const EffectContext<T>& c, JointSignals<T>* s) const {
     JointSignals<T>& own = s[*c.joint];
-    const T slip = own.motor_rate / c.p[2];
-    const T forward = c.p[1] * max(T(0.0), min(T(1.0), T(T(1.0) - slip)));
-    const T backward = c.p[1] * max(T(0.0), min(T(1.0), T(T(1.0) + slip)));
+    const T speed_ratio = own.motor_rate / c.p[2];
+    const T forward = c.p[1] * max(T(0.0), min(T(1.0), T(T(1.0) - speed_ratio)));
+    const T backward = c.p[1] * max(T(0.0), min(T(1.0), T(T(1.0) + speed_ratio)));
     const T torque = own.motor_torque;
     own.motor_torque -= c.p[0] * (torque - max(T(-backward), min(forward, torque)));
   }

@@ -1,4 +1,4 @@
-#include "estimators/distributions.h"
+#include "model/statistics/distributions.h"
 
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/chi_squared.hpp>

@@ -1,10 +1,10 @@
 // The loops inside a body run to their end while another body throws.
-#include "evaluation/first_failure.h"
+#include "model/machine/first_failure.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <chrono>
@@ -13,8 +13,6 @@
 
 namespace halyard {
 namespace {
-
-namespace tbb = oneapi::tbb;
 
 /// At most 10 s, if the machine never runs two bodies at once.
 void wait_for(const std::atomic<bool>& flag) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <oneapi/tbb/parallel_for.h>
+#include <tbb/parallel_for.h>
 
 #include <atomic>
 #include <cstddef>
@@ -43,7 +43,7 @@ class FirstFailure {
 template <class Body>
 void for_each_in_parallel(std::size_t count, const Body& body) {
   FirstFailure failure;
-  oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { failure.keep(i, [&] { body(i); }); });
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { failure.keep(i, [&] { body(i); }); });
   failure.rethrow();
 }
 
