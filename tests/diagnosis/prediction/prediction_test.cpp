@@ -161,6 +161,19 @@ TEST(Prediction, AHypothesisThatCannotBeIntegratedSaysSoAndLeavesItsNeighboursAl
   }
 }
 
+TEST(Prediction, AHypothesisWithANumberThatIsNoneSharesItsMotionWithNoOther) {
+  const ArmModel model = first_joints(2);
+  const Record record = make_records(unquantised_log(model, 4), model, {})[0];
+  Hypothesis right{model.nominal, {}}, none = right;
+  none.nominal.joint[0].stiffness = NAN;
+  EXPECT_FALSE(predict(record, {none}, 1)[0].finite);
+  for (const bool is_first : {true, false}) {
+    const auto both = predict(record, is_first ? std::vector{none, right} : std::vector{right, none}, 1);
+    EXPECT_EQ(both[0].finite, !is_first);
+    EXPECT_EQ(both[1].finite, is_first);
+  }
+}
+
 TEST(Prediction, OfARigidDriveNeedsNoLinkBesideTheRotor) {
   ArmModel model = first_joints(1);
   JointParameters<double>& j = model.nominal.joint[0];
