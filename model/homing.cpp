@@ -64,6 +64,8 @@ void home_one(Log& log, const KnownArm& known, int k, bool motor) {
   double end = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < log.size() && log.time[i] <= end; ++i) {
     latest.see(log, i);
+    const bool is_new = !log.joint_position[k].empty() && !std::isnan(log.joint_position[k][i]);
+    if (!is_new) continue;  // the motor has moved since an older reading
     const double z =
         motor ? latest.motor(k) - told_of_motor(latest, known, k)
               : latest.joint(k) - by_motors(latest, known)(k) - known.parameters.joint[k].joint_encoder_offset;

@@ -59,8 +59,9 @@ namespace halyard {
 #else
 #define HALYARD_CHECKED ""
 #endif
-/// Compiler, its C++ ABI, and the standard library whose strings and vectors cross the boundary.
-inline constexpr char kEffectCompiler[] =
+/// Compiler, its C++ ABI, and the standard library whose strings and vectors cross the boundary. Each module has a copy
+/// of its own, also one without hidden visibility.
+constexpr char kEffectCompiler[] =
     HALYARD_COMPILER ", C++ ABI " HALYARD_TEXT(__GXX_ABI_VERSION) ", " HALYARD_LIBRARY HALYARD_CHECKED;
 #undef HALYARD_CHECKED
 #undef HALYARD_LIBRARY

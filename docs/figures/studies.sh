@@ -53,13 +53,15 @@ draw_trials() {
 figure blind_trials hours bench
 figure_blind_trials() {
   cat <<'TABLE'
-From `halyard_blind_trials --seed 20271402 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --out DIR`; N
-is 24 for clean arms, 13 for one effect, 5 for the other kinds. There are motors only for clean arms and one effect:
+From `halyard_blind_trials --seed 20271501 --arms raven2 --off 1 --kind KIND --sensors SENSORS --trials N --out DIR`; N
+is 30 for clean arms and one effect, 16 for the other kinds (15 for three effects with poor sensors). There are motors
+only for clean arms and one effect:
 TABLE
-  draw_trials 20271402 1 out/trials <<'DRAWS'
-24 clean good,poor,motors
-13 effect good,poor,motors
-5 two_at_joint,three,form,outside good,poor
+  draw_trials 20271501 1 out/trials <<'DRAWS'
+30 clean,effect good,poor,motors
+16 two_at_joint,form,outside good,poor
+16 three good
+15 three poor
 DRAWS
 }
 

@@ -5,6 +5,7 @@
 
 #include "evaluation/judgement/error_statistics.h"
 #include "evaluation/run/sensor_readings.h"
+#include "model/homing.h"
 
 namespace halyard {
 namespace {
@@ -23,7 +24,8 @@ EstimatorErrors errors_of(const std::string& name, const ArmModel& model, const 
   std::vector<double> nis;
   try {
     for (const auto& [held, from] : logs) {
-      const Log& log = *held;
+      Log log = *held;
+      home_encoders(log, model);  // unknown zeros are those that this model gives
       const EstimatorRun run = run_contained(name, model, log, {.use_joint_torque = true}, containment);
       const Signals readings = sensor_readings(model, run);
       const std::size_t first = first_counted_sample(log.time, std::max(kSkip, from - log.time.front()));

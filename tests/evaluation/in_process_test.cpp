@@ -14,6 +14,7 @@
 #include "evaluation/studies/diagnosis_evaluation.h"
 #include "evaluation/studies/identification_study.h"
 #include "evaluation/sweep/sweep_run.h"
+#include "model/homing.h"
 #include "plant/simulate.h"
 #include "tests/support/environment.h"
 #include "tests/support/message_of.h"
@@ -121,6 +122,21 @@ TEST_F(InProcess, AStudyOfAnIdentificationNeedsNoWorker) {
   const Log log = log_of(3.1);  // identify() needs 3 s
   expect_runs(study_identification(scenario.robot, {log}, log, {"joint2.coupling.joint1"}, {}, {.in_process = true})
                   .estimators);
+}
+
+TEST_F(InProcess, EachModelHasItsOwnZerosOnAHoldOut) {
+  ArmModel revised = scenario.robot;
+  for (int k = 0; k < revised.n(); ++k) revised.nominal.joint[k].motor_zero_known = false;
+  ArmModel given = revised;
+  given.nominal.joint[0].capstan_radius *= 1.05;
+  Log by_given = log_of(1), by_revised = by_given;
+  home_encoders(by_given, given);
+  home_encoders(by_revised, revised);
+  const auto rms = [&](const Log& log) {
+    return errors_of("kinematics", revised, {{&log, 0}}, {.in_process = true}).rms.at(0);
+  };
+  EXPECT_NE(by_given.motor_position[0], by_revised.motor_position[0]);
+  EXPECT_NEAR(rms(by_given), rms(by_revised), 1e-9);
 }
 
 TEST_F(InProcess, TheInnovationsOfAHoldOutCountFromItsStart) {

@@ -43,6 +43,16 @@ TEST(Homing, WaitsForTheFirstReadingOfTheJointsSensor) {
   }
 }
 
+TEST(Homing, TakesNoReadingThatIsOlderThanTheMotors) {
+  const ArmModel model = arm_with_unknown_zero();
+  const Log read = log_with_late_sensor(model, 0);
+  Log homed = read;
+  for (std::size_t i = 0; i < read.size(); ++i)
+    if (i % 10 != 0) homed.joint_position[0][i] = std::numeric_limits<double>::quiet_NaN();
+  home_encoders(homed, model);
+  EXPECT_NEAR(read.motor_position[0][0] - homed.motor_position[0][0], kZero, 1e-9);
+}
+
 // The sensor of the joint knows nothing of the ratio, so that the motor's zero depends on the ratio that is assumed.
 TEST(Homing, KnowsTheChangesThatEffectsMake) {
   ArmModel model = arm_with_unknown_zero();
