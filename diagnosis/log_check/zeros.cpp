@@ -71,8 +71,20 @@ double allowed_offset(const LogUnderCheck& c, int k) {
   return std::min(c.rule.zero * c.range(k), reach_of(c, "encoder_offset", "offset", k));
 }
 
+/// Of a joint whose motor's zero is taken from this very sensor: only the joint's range can tell that it is wrong.
+void check_zero_of_reference(LogUnderCheck& c, const SampledMotion& m, int k) {
+  const double read = median(m.joint[k]);
+  if (beyond(c, k, read) > c.rule.outside)
+    c.suspect(
+        column_name(&Log::joint_position, k),
+        fmt::format("is {} in the median, outside the joint's range, {}", c.position(k, read), c.range_in_words(k)),
+        "check the zero of this column, and whether it is that of another joint, or correct the range in the "
+        "model: the motor's unknown zero is taken from it");
+}
+
 void check_zero(LogUnderCheck& c, const SampledMotion& m, int k) {
   const JointParameters<double>& j = c.model.nominal.joint[k];
+  if (j.joint_zero_known && !j.motor_zero_known) check_zero_of_reference(c, m, k);
   if (!(c.range(k) > 0) || m.expected[k].empty()) return;
   const std::string motor = column_name(&Log::motor_position, k), joint = column_name(&Log::joint_position, k);
   const double expected = median(m.expected[k]), off = median_mismatch(m, k);

@@ -279,11 +279,13 @@ TEST(TorqueCheck, TakesNoTorqueForClippedThatStopsWithinATwentiethOfTheModelsLim
 }
 
 /// What is told of the zeros of a motor and a joint that stand there. The joint's range is 0 to 1.571 rad.
-LogFinding zero_told(double by_motor, std::optional<double> by_joint) {
+LogFinding zero_told(double by_motor, std::optional<double> by_joint, bool motor_zero_known = true) {
   Log log = log_along(1, 100, [=](double) { return by_motor; });
   if (by_joint) log.joint_position[0].assign(log.size(), *by_joint);
   else log.joint_position[0].clear();
-  const std::vector<LogFinding> findings = found_by(check_zeros, log, first_joints(1));
+  ArmModel model = first_joints(1);
+  model.nominal.joint[0].motor_zero_known = motor_zero_known;
+  const std::vector<LogFinding> findings = found_by(check_zeros, log, model);
   EXPECT_LE(findings.size(), 1u) << lines_of(findings);
   return findings.empty() ? LogFinding{} : findings[0];
 }
@@ -321,6 +323,14 @@ TEST(ZeroCheck, TellsTheZeroOfEachMotorAlthoughTheOthersAreWrongToo) {
     EXPECT_NEAR(std::stod(findings[k].remedy.substr(at + key.size())), first[k], 2) << k;
     EXPECT_NE(findings[k].remedy.find("motor_offset=\"unknown\""), std::string::npos);
   }
+}
+
+TEST(ZeroCheck, TellsASensorOutsideTheRangeAlsoIfItGivesTheMotorsZero) {
+  const LogFinding off = zero_told(0.6, 2.1, false);
+  EXPECT_EQ(off.column, "joint_position_1");
+  EXPECT_EQ(off.what, "is 2.1 rad (120.3 deg) in the median, outside the joint's range, 0 to 1.571 rad (0 to 90 deg)");
+  EXPECT_EQ(zero_told(0.6, 1.9, false).what, "");
+  EXPECT_EQ(zero_told(5, std::nullopt, false).what, "");
 }
 
 TEST(ZeroCheck, TellsAMotorThatPutsItsJointAQuarterOfARangeOutside) {
