@@ -7,7 +7,9 @@ install_packages \
   libsimbody-dev libsundials-dev libeigen3-dev libtinyxml2-dev libcli11-dev libfmt-dev \
   nlohmann-json3-dev libtbb-dev libboost-math-dev libceres-dev libjs-chart.js libgtest-dev
 
-# Also where a build exists: a changed preset takes effect.
-cmake --preset "$1" >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
-rm -f build-configure.log
+# Again if the presets have changed since.
+if [ ! "build/$1/build.ninja" -nt CMakePresets.json ]; then
+  cmake --preset "$1" >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
+  rm -f build-configure.log
+fi
 [ $# -lt 2 ] || cmake --build --preset "$2"
