@@ -129,7 +129,7 @@ SeparatingMotion separating_motion(const Scenario& given, const Log& given_log, 
       tried[i].log = planned_log(random_motion(given, i + 1), joint_sensor);
       tried[i].separation = separation(given.robot, {tried[i].log}, first, second);
     } catch (const std::system_error&) {
-      throw;
+      throw;  // of this machine, and not of the motion
     } catch (const std::runtime_error&) {
       tried[i].separation.cosine = 1;  // a motion that the arm cannot follow, or that shows nothing, is none
     }

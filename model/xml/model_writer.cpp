@@ -1,8 +1,4 @@
-#include <tinyxml2.h>
-
 #include <algorithm>
-#include <initializer_list>
-#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -11,6 +7,7 @@
 #include "model/model_file.h"
 #include "model/xml/arm_words.h"
 #include "model/xml/xml_reader.h"
+#include "model/xml/xml_writer.h"
 #include "transmission/arm_fields.h"
 
 namespace halyard {
@@ -18,39 +15,10 @@ namespace {
 
 using Joint = JointParameters<double>;
 
-std::string list(std::span<const double> values) {
-  std::string text;
-  for (const double value : values) text.append(text.empty() ? "" : " ").append(exact_text(value));
-  return text;
-}
-
-class Writer {
- public:
-  void open(const char* tag) { printer_.OpenElement(tag); }
-  void close() { printer_.CloseElement(); }
-  void attribute(const char* name, const std::string& text) { printer_.PushAttribute(name, text.c_str()); }
-  void attribute(const char* name, double value) { attribute(name, exact_text(value)); }
-  void text(const std::string& text) { printer_.PushText(text.c_str()); }
-
-  struct Number {
-    const char* name;
-    double value;
-  };
-  void element(const char* tag, std::initializer_list<Number> numbers) {
-    open(tag);
-    for (const Number& number : numbers) attribute(number.name, number.value);
-    close();
-  }
-  std::string result() const { return printer_.CStr(); }
-
- private:
-  tinyxml2::XMLPrinter printer_;
-};
-
 /// The attributes of an element that have a joint's fields of that part.
 class FieldWriter {
  public:
-  FieldWriter(Writer& xml, std::string_view part, Drive drive) : xml_(xml), part_(part), drive_(drive) {}
+  FieldWriter(XmlWriter& xml, std::string_view part, Drive drive) : xml_(xml), part_(part), drive_(drive) {}
 
   template <class Value>
   void operator()(const ArmField& field, const Value& value) {
@@ -67,24 +35,24 @@ class FieldWriter {
     } else {
       std::vector<double> entries;
       for_each_entry([&](double entry) { entries.push_back(entry); }, value);
-      xml_.attribute(name.c_str(), list(entries));
+      xml_.attribute(name.c_str(), entries);
     }
   }
 
  private:
-  Writer& xml_;
+  XmlWriter& xml_;
   std::string_view part_;
   Drive drive_;
   bool zero_known_ = true;
 };
 
-void write_fields(Writer& xml, const char* part, const Joint& j) {
+void write_fields(XmlWriter& xml, const char* part, const Joint& j) {
   xml.open(part);
   for_each_joint_field(FieldWriter(xml, part, j.drive), j);
   xml.close();
 }
 
-void write_drive(Writer& xml, const Joint& j, int k, const ControllerParameters& controller) {
+void write_drive(XmlWriter& xml, const Joint& j, int k, const ControllerParameters& controller) {
   write_fields(xml, "motor", j);
   write_fields(xml, j.drive == Drive::rigid ? "rigid" : "cable", j);
   for (int inboard = 0; inboard < k; ++inboard) {
@@ -94,7 +62,7 @@ void write_drive(Writer& xml, const Joint& j, int k, const ControllerParameters&
   xml.element("controller", {{"kp", controller.kp}, {"kd", controller.kd}, {"torque_limit", controller.torque_limit}});
 }
 
-void write_joint(Writer& xml, const Joint& j, int k, const JointDescription& description) {
+void write_joint(XmlWriter& xml, const Joint& j, int k, const JointDescription& description) {
   xml.open("joint");
   xml.attribute("name", description.name);
   for_each_joint_field(FieldWriter(xml, "", j.drive), j);
@@ -111,20 +79,20 @@ void write_joint(Writer& xml, const Joint& j, int k, const JointDescription& des
   xml.close();
 }
 
-void write_arm_fields(Writer& xml, const ArmParameters<double>& nominal) {
+void write_arm_fields(XmlWriter& xml, const ArmParameters<double>& nominal) {
   const auto write = [&](const ArmField& field, const auto& value) {
     if constexpr (std::is_array_v<std::remove_reference_t<decltype(value)>>) {
       const std::string part(field.part), name(field.name);
       xml.open(part.c_str());  // the printer keeps the pointer until the element is closed
-      if (name.empty()) xml.text(list(value));
-      else xml.attribute(name.c_str(), list(value));
+      if (name.empty()) xml.text(value);
+      else xml.attribute(name.c_str(), value);
       xml.close();
     }
   };
   for_each_arm_field(write, nominal);
 }
 
-void write_effects(Writer& xml, const ArmModel& model) {
+void write_effects(XmlWriter& xml, const ArmModel& model) {
   if (model.effects.empty()) return;
   xml.open("effects");
   for (const PlacedEffect& placed : model.effects) {
@@ -138,7 +106,7 @@ void write_effects(Writer& xml, const ArmModel& model) {
   xml.close();
 }
 
-void write_source(Writer& xml, const ColumnSource& source) {
+void write_source(XmlWriter& xml, const ColumnSource& source) {
   xml.attribute("from", source.column);
   if (source.electric_unit.empty()) {
     xml.attribute("scale", source.scale);
@@ -150,7 +118,7 @@ void write_source(Writer& xml, const ColumnSource& source) {
   if (source.wrap > 0) xml.attribute("wrap", source.wrap);
 }
 
-void write_columns(Writer& xml, const ColumnMap& columns) {
+void write_columns(XmlWriter& xml, const ColumnMap& columns) {
   if (columns.sources().empty()) return;
   xml.open("columns");
   for (const auto& [name, source] : columns.sources()) {
@@ -166,7 +134,7 @@ void write_columns(Writer& xml, const ColumnMap& columns) {
 }  // namespace
 
 std::string model_to_xml(const ArmModel& model) {
-  Writer xml;
+  XmlWriter xml;
   xml.open("arm");
   xml.attribute("name", model.name);
   write_arm_fields(xml, model.nominal);
